@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from array import array
 from collections import deque
 from math import inf
 from typing import Any, ClassVar
@@ -18,6 +19,8 @@ from solepath.foot.stance.stance import Load, Stance
 from solepath.saving.codec import load, save
 from solepath.testing.promises import violations
 from solepath.types import Quat, Vec3
+from solepath.types.attrs import ROW_SIZE
+from solepath.types.doubles import Doubles, doubles
 from solepath.types.vector import IDENTITY
 
 OWN_RECIPE = evolve(recipes.DEFAULT, name="mine", detector=StillDetector(), corrector=Resets(), cues=ByMotion())
@@ -131,6 +134,32 @@ def test_a_bounded_window_stays_bounded_after_it_was_saved() -> None:
     for most, items in ((8, None), (2, [1.0, 2.0, 3.0]), (-1, []), (True, [1.0]), ("8", [])):
         with pytest.raises(SnapshotError):
             load(RecentRates, saved | {"rates": {"maxlen": most, "is": items}})
+
+
+@define
+class Sums:
+    by_cell: Doubles = field(factory=doubles)
+    extremes: Doubles = field(factory=doubles, metadata={ROW_SIZE: 2})
+
+
+@define
+class Counts:
+    counts: array  # type: ignore[type-arg]
+
+
+@define
+class Rows:
+    rows: list[float] = field(factory=list, metadata={ROW_SIZE: 2})
+
+
+def test_doubles_come_back_as_they_were_and_other_arrays_are_refused_before_their_values_change() -> None:
+    one = Sums(doubles([1, 2.5]), doubles([0.1, 7e300]))
+    loaded = load(Sums, json.loads(json.dumps(save(one))))
+    assert loaded == one and loaded.by_cell.typecode == "d"
+    with pytest.raises(TypeError, match=r"Counts\.counts: <class 'array.array'> is no .*Doubles"):
+        save(Counts(array("q", [2**62 + 1])))
+    with pytest.raises(TypeError, match=r"Rows\.rows: only bytes and Doubles have a row size"):
+        save(Rows())
 
 
 @define

@@ -26,7 +26,7 @@ from ..events.activity import Ride
 from ..foot.view import FootView
 from ..types import Foot, Site
 from ..types.attrs import ROW_SIZE, define, evolve, field, state, stateful
-from ..types.doubles import Doubles, doubles
+from ..types.doubles import Doubles, doubles, pairs
 from ..types.vector import to_float32
 from .part import HeightShift, Inputs, Outputs, Part, PartOutput, Replacement
 
@@ -334,8 +334,7 @@ class Altitude(Part):
         is_lift = isinstance(ride, LiftRidden)
         least_height = MIN_RIDE_HEIGHT if is_lift else MIN_ESCALATOR_HEIGHT
         least_speed = MIN_RIDE_SPEED if is_lift else MIN_ESCALATOR_SPEED
-        strides = zip(self.strides[::2], self.strides[1::2], strict=True)
-        stride_count = sum([start > t_start and end < t_end for start, end in strides])
+        stride_count = sum([start > t_start and end < t_end for start, end in pairs(self.strides)])
         return (
             stride_count < 2 and abs(height) >= least_height and least_speed <= abs(height) / duration <= MAX_RIDE_SPEED
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain, islice
 from math import acos, hypot, sqrt
 from typing import NamedTuple
 
@@ -9,7 +10,7 @@ from ..events import Flaw, StrideFeatures, StrideTaken
 from ..events.foot import LONGEST_HARMLESS_GAP, is_harmless
 from ..types import Foot, Quat, Vec2, Vec3
 from ..types.attrs import ROW_SIZE, define, field
-from ..types.doubles import Doubles, doubles
+from ..types.doubles import Doubles, doubles, pairs
 from ..types.vector import GRAVITY, IDENTITY, SPLIT, UP, ZERO, dot, heading_turned, rotate_back, sub, to_float32
 from .navigate.corrector import Corrector
 from .rhythm import follow
@@ -321,7 +322,7 @@ class StrideBuilder:
         x, y = cop
         self.cop.extend((to_float32(x), to_float32(y)))
         if len(self.cop) > 2 * MOST_COP_POINTS:
-            self.cop = doubles([value for k, value in enumerate(self.cop) if k % 4 < 2])
+            self.cop = doubles(chain.from_iterable(islice(pairs(self.cop), 0, None, 2)))
             self.cop_interval *= 2
 
     def finish(self, t: float, known_at: float, corrector: Corrector, world: World, rise: float) -> StrideTaken | None:
@@ -375,7 +376,7 @@ class StrideBuilder:
                 toe_off_angle=None if self.toe_off_pitch is None else self.toe_off_pitch - self.flat_pitch,
                 heel_strike_angle=self._heel_strike_angle(),
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
-                cop=tuple(zip(self.cop[::2], self.cop[1::2], strict=True)),
+                cop=tuple(pairs(self.cop)),
                 error_index=corrector.error_index,
                 longest_rest=self.longest_rest[0],
                 rest_force=sqrt(self.longest_rest[1] / self.longest_rest[0]) if self.longest_rest[0] > 0.0 else None,

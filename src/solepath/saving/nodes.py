@@ -137,16 +137,16 @@ _LIMIT = MaybeNode(NumberNode(int, 1))
 
 @frozen(eq=False)
 class RowNode:
-    """A tuple, list, deque or array of doubles (`kind`) of any length, whose items have the node `of`.
+    """A tuple, list, deque or `Doubles` (`kind`) of any length, whose items have the node `of`.
 
     A deque with a maxlen, which annotations cannot declare, is an object with the keys "maxlen" and "is" as JSON."""
 
-    kind: type
+    kind: Any
     of: Node
     made: bool = False
     """True if the holder makes the items again."""
     row_size: int = field(default=1, repr=False)
-    """Number of items in each row, of which an array of doubles holds a whole number."""
+    """Number of items in each row, of which `Doubles` hold a whole number."""
 
     def save(self, value: Any) -> Json:
         items = [self.of.save(item) for item in value]

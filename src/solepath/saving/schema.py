@@ -1,7 +1,7 @@
 """Schema of a record, from the type annotations of its class.
 
 A record is an attrs class. A field may be a float, int, bool, string, bytes, enum member, another record, an optional
-of one of these, or a tuple, list, deque, dict or Counter of these, or an array of floats. A record may be generic.
+of one of these, or a tuple, list, deque, dict or Counter of these, or `Doubles`. A record may be generic.
 Nothing else can be saved: generators, closures, rebound methods and arrays of numpy cannot.
 
 An annotation that is a Protocol is *open*: the value is a record of any class. It is saved with the name of its class,
@@ -35,7 +35,7 @@ from typing import Any
 
 import attrs
 
-from ..types.attrs import MADE_AGAIN, NOT_SAVED, ROW_SIZE
+from ..types.attrs import MADE_AGAIN, NOT_SAVED, ROW_SIZE, evolve
 from ..types.doubles import Doubles
 from ..types.registry import TABLE, load
 from .nodes import (
@@ -55,7 +55,6 @@ from .nodes import (
 
 NUMBERS = (float, int, bool)
 """Kinds of numbers, in the order of their streams."""
-_FLOAT = NumberNode(float, 0)
 
 
 class Late:
@@ -166,7 +165,9 @@ def _field(one: Any, hint: Any, made: bool) -> Node | None:
     if mark == NOT_SAVED["saving"] or (made and one.init and not has_state(hint)):
         return None
     if row_size := one.metadata.get(ROW_SIZE):
-        return DataNode(bytes, row_size) if hint is bytes else RowNode(Doubles, _FLOAT, row_size=row_size)
+        if hint not in (bytes, Doubles):
+            raise TypeError("only bytes and Doubles have a row size")
+        return evolve(_node(hint, made), row_size=row_size)
     if not made or one.init or mark == MADE_AGAIN["saving"]:
         return _node(hint, made)
     kinds = _kinds(hint)
@@ -193,7 +194,7 @@ def _node(hint: Any, made: bool) -> Node:
     if make := getattr(hint, "_make", None):
         return TupleNode(tuple([_node(item, made) for item in typing.get_type_hints(hint).values()]), make)
     if hint is Doubles:
-        return RowNode(Doubles, _FLOAT)
+        return RowNode(Doubles, NumberNode(float, 0))
     if origin in (tuple, list, deque):
         return RowNode(origin, _node(arguments[0], made), made)
     if origin in (dict, Counter):
@@ -202,7 +203,7 @@ def _node(hint: Any, made: bool) -> Node:
     if hint in (tuple, list, deque, dict):
         what = "dict[str, float]" if hint is dict else f"{hint.__name__}[float]"
         raise TypeError(f"its type does not say what is in it; write {what}, or whatever it is")
-    raise TypeError(f"{hint!r} is no number, string, enum, bytes, tuple, list, deque, array, dict or record")
+    raise TypeError(f"{hint!r} is no number, string, enum, bytes, tuple, list, deque, dict, Doubles or record")
 
 
 def _union(hint: Any, made: bool) -> Node:

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
+from typing import NewType
 
-if TYPE_CHECKING:
-    Doubles = array[float]
-else:
-    Doubles = array  # before Python 3.12, an array cannot be subscripted at run time
+Doubles = NewType("Doubles", "array[float]")
+"""An array with the typecode `d`, as `doubles` makes it. It may hold rows of several numbers one after the other."""
 
 
 def doubles(values: Iterable[float] = ()) -> Doubles:
     """Return the numbers as an array."""
-    return array("d", values)
+    return Doubles(array("d", values))
+
+
+def pairs(values: Doubles) -> Iterator[tuple[float, float]]:
+    """Return the numbers as rows of two; their count is even."""
+    one_by_one = iter(values)
+    return zip(one_by_one, one_by_one, strict=True)

@@ -80,8 +80,8 @@ class Activities(ActivityPart):
     flights: Flights = state(factory=Flights)
     held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
-    strides: list[tuple[FlightStride, float]] = state(factory=list)
-    """Strides whose activity is not known yet, each with the time at which it was known, s."""
+    strides: list[FlightStride] = state(factory=list)
+    """Strides whose activity is not known yet."""
     spoilt: list[Foot] = state(factory=list)
     """Feet whose data cannot be right. Beside one whose data are right they say nothing about the activity."""
 
@@ -287,7 +287,7 @@ class Activities(ActivityPart):
     def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
         """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
         self.walked = True
-        self.strides.append((FlightStride.of(stride), stride.known_at))
+        self.strides.append(FlightStride.of(stride))
         del self.strides[:-MAX_WAITING_STRIDES]
         length, rise = min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, integrated_rise(stride)))
         self.report.strides.add(stride, length, rise)
@@ -313,12 +313,12 @@ class Activities(ActivityPart):
         t_judged = self._time(self.next_block)
         best = self.hypotheses.best
         events: list[Event] = []
-        while self.strides and 0.5 * (self.strides[0][0].t_start + self.strides[0][0].t_end) < t_judged:
-            stride, stride_known_at = self.strides.pop(0)
+        while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < t_judged:
+            stride = self.strides.pop(0)
             middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
             activity = None if best is None else activity_at(best.path, middle, None)
             if activity not in GAITS:
                 activity = self.report.strides.gait(stride.t_start, stride.t_end)
             direction = STAIR_DIRECTIONS.get(activity, 0)
-            events += self.flights.add_stride(stride, direction, max(known_at, stride_known_at))
+            events += self.flights.add_stride(stride, direction, max(known_at, stride.known_at))
         return events + self.flights.advance(t, known_at)

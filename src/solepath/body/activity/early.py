@@ -103,15 +103,12 @@ class ActivityReport:
         return newest
 
     def _trim(self, known_until: float) -> None:
-        """Drop what no later report needs; what is known up to `known_until`, s, stays as it is."""
-        is_later, self.known_until = known_until > self.known_until, max(self.known_until, known_until)
+        """Drop what no later report needs, when it is known that the newest activity goes on up to `known_until`, s."""
+        self.known_until = max(self.known_until, known_until)
         while len(self.settled) > 1 and self.settled[1][0].t <= self.known_until:
             self.settled.pop(0)
-        if is_later:
-            rides = [ride.t for ride, _ in [*self.rides, *self.settled] if ride.activity in ELEVATOR_GOES_UP]
-            self.strides.drop_before(
-                max(min([self.known_until, *rides]), self.known_until - LONGEST_RIDE) - LONGEST_TURN
-            )
+        rides = [ride.t for ride, _ in [*self.rides, *self.settled] if ride.activity in ELEVATOR_GOES_UP]
+        self.strides.drop_before(max(min([self.known_until, *rides]), self.known_until - LONGEST_RIDE) - LONGEST_TURN)
 
     def _report_rides(self, now: float, known_at: float, ending: bool) -> list[Event]:
         """Return the rides whose strides are all known.

@@ -68,19 +68,24 @@ class FlightStride(NamedTuple):
     """What flights need of a stride."""
 
     foot: Foot
+    """Foot that made the stride."""
     t_start: float
     """Start of the stride, s."""
     t_end: float
     """End of the stride, s."""
-    height: float
-    """Height change, m."""
+    height_change: float
+    """Height at the end above that at the start, m."""
+    known_at: float
+    """Time at which the stride was known, s."""
     is_flawed: bool
     """Flag: the stride has flaws."""
 
     @classmethod
     def of(cls, stride: StrideTaken) -> FlightStride:
         """Return what flights need of `stride`."""
-        return cls(stride.foot, stride.t_start, stride.t_end, stride.height_change, bool(stride.flaws))
+        return cls(
+            stride.foot, stride.t_start, stride.t_end, stride.height_change, stride.known_at, bool(stride.flaws)
+        )
 
 
 @define
@@ -132,7 +137,7 @@ class Flights:
         """Add a stride of either foot that is known at `known_at`, s, and return the flights that it ends.
 
         `direction` is 1 upstairs, -1 downstairs, 0 level, None when it could not be judged."""
-        foot, height = self.feet[stride.foot], stride.height
+        foot, height = self.feet[stride.foot], stride.height_change
         trusted = direction is not None and is_stair_rise(height, stride.is_flawed)
         events: list[FlightClimbed] = []
         if direction:
@@ -157,7 +162,7 @@ class Flights:
         return events
 
     def _add_stair_stride(self, stride: FlightStride, direction: int, trusted: bool) -> None:
-        foot, height = self.feet[stride.foot], stride.height
+        foot, height = self.feet[stride.foot], stride.height_change
         self.t_end = max(self.t_end, stride.t_end)
         self.level_stride_count = 0
         self.stride_count += 1

@@ -33,8 +33,8 @@ LONGEST_INTERVAL = 1.0 / 40.0
 """Longest mean interval between samples with which the velocity of a stride certainly closes, s."""
 BLOCK = 32
 """Number of samples that are examined together, because this costs less than one by one."""
-ROW = 7
-"""Number of numbers of a sample: as doubles in one array they take a fifth of the memory of tuples."""
+SAMPLE_SIZE = 7
+"""Count of the numbers of a sample: its time, specific force and angular rate."""
 EXAMINED_AGAIN = 300.0
 """Time after which axes and gravity are examined once more, s."""
 UNUSABLE_TIME = 0.5
@@ -47,7 +47,7 @@ STUCK_STRIDES = 3
 class SensorCheck:
     """The checks of the sensors of one foot."""
 
-    rows: Doubles = field(factory=doubles, metadata={ROW_SIZE: ROW})
+    rows: Doubles = field(factory=doubles, metadata={ROW_SIZE: SAMPLE_SIZE})
     """Numbers of the samples since the last block: of each the time, the specific force and the angular rate."""
     rates: RateCheck = field(factory=RateCheck)
     acc_range: RangeCheck = field(factory=RangeCheck)
@@ -101,7 +101,7 @@ class SensorChecks(Part):
         if view is not None and (acc := view.sample.acc) is not None and (gyro := view.sample.gyro) is not None:
             check = self.feet[view.foot]
             check.rows.extend((view.t, *acc, *gyro))
-            if len(check.rows) >= BLOCK * ROW:
+            if len(check.rows) >= BLOCK * SAMPLE_SIZE:
                 pressed = view.pressed
                 check.in_newtons = pressed is not None and pressed.in_newtons
                 outputs += self._report(view.foot, view.t, view.known_at, _examine(check, view.gyro_bias))
@@ -163,7 +163,7 @@ def _is_new(check: SensorCheck, finding: Finding) -> bool:
 
 def _examine(check: SensorCheck, gyro_bias: Vec3) -> list[Finding | None]:
     """Examine the block of samples and return what it shows; the gyroscope has the bias `gyro_bias`, rad/s."""
-    times, *axes_of_all = [check.rows[k::ROW] for k in range(ROW)]
+    times, *axes_of_all = [check.rows[k::SAMPLE_SIZE] for k in range(SAMPLE_SIZE)]
     accs, gyros = [*zip(*axes_of_all[:3], strict=True)], [*zip(*axes_of_all[3:], strict=True)]
     acc_ends, gyro_ends = find_extremes(accs), find_extremes(gyros)
     acc_range = max(acc_ends[0] + acc_ends[1], acc_ends[2] + acc_ends[3], acc_ends[4] + acc_ends[5])
@@ -223,7 +223,7 @@ def _wrong_unit(check: SensorCheck, event: SampleRejected) -> Finding | None:
     A foot that has usable samples keeps no count, because a rejected sample changes no state of it."""
     if event.defect is None:
         return None
-    used_at = check.rows[-ROW] if check.rows else check.rates.t
+    used_at = check.rows[-SAMPLE_SIZE] if check.rows else check.rates.t
     since = check.unusable_since if used_at is None else used_at
     if since is None:
         check.unusable_since = event.t

@@ -113,7 +113,7 @@ class Parameter(ValueEnum):
 
 MEAN_PARAMETERS: tuple[Parameter, ...] = tuple([one for one in Parameter if one is not Parameter.OFF_PHASE])
 """The fields of StrideFigures."""
-FIGURES_OF = attrgetter(*[one.value for one in MEAN_PARAMETERS])
+_get_parameters = attrgetter(*[one.value for one in MEAN_PARAMETERS])
 """Function that returns their values of a GaitCycleMeasured."""
 BETWEEN_FEET = (
     Parameter.STEP_TIME,
@@ -181,7 +181,7 @@ class ParameterMeans:
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """Add a stride; older strides fade after `memory` strides."""
         means = self.feet[stride.foot]
-        values = [*zip(MEAN_PARAMETERS, FIGURES_OF(stride), strict=True)]
+        values = [*zip(MEAN_PARAMETERS, _get_parameters(stride), strict=True)]
         if stride.phase is not None:
             values.append((Parameter.OFF_PHASE, abs(stride.phase - 0.5)))
         for parameter, value in values:

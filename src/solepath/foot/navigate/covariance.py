@@ -35,8 +35,8 @@ PAIRS = [
     if rows != columns or i <= j
 ]
 """Pair of states of each number of a Covariance."""
-HEIGHTS = [pair.count(2) for pair in PAIRS]
-"""How often the height is in each pair."""
+HEIGHT_COUNTS = [pair.count(2) for pair in PAIRS]
+"""How often the height, state 2, is in each pair."""
 HEIGHT = PAIRS.index((2, 2))
 """Index of the variance of the height in a Covariance."""
 
@@ -275,4 +275,4 @@ def constrain_height(covariance: Covariance, remaining_share: float) -> Covarian
     P <- D P D, D = diag(1, 1, d, 1, ...) with d^2 = `remaining_share`. Other variances stay; the covariances with the
     height shrink."""
     factors = (1.0, sqrt(remaining_share), remaining_share)
-    return tuple([factors[n] * p for n, p in zip(HEIGHTS, covariance, strict=True)])
+    return tuple([factors[n] * p for n, p in zip(HEIGHT_COUNTS, covariance, strict=True)])
