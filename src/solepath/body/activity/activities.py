@@ -77,6 +77,10 @@ class Activities(ActivityPart):
     """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
     stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
+    has_new_cue: bool = False
+    """Flag: that cue was not in a report yet."""
+    waits: bool = False
+    """Flag: a block has ended or a stride has a new cue, and neither was judged yet."""
     flights: Flights = state(factory=Flights)
     held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
@@ -143,6 +147,8 @@ class Activities(ActivityPart):
                     side.close()
                     self.report.strides.tracked = self.report.strides.tracked or side.tracked
                     side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
+                    self.waits = True
+                if self.waits and not any([isinstance(event, StrideTaken) for event in events]):
                     outputs += self._judge(t, view.known_at)
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None)
             if events:
@@ -152,7 +158,7 @@ class Activities(ActivityPart):
                 for event in events:
                     self.report.strides.add_event(event, view.attitude)
                     if isinstance(event, StrideTaken):
-                        outputs += self._add_stride(event, floor(block_number))
+                        self._add_stride(event, floor(block_number))
         return outputs
 
     def _take_held(self, now: float) -> list[PartOutput]:
@@ -200,12 +206,15 @@ class Activities(ActivityPart):
         return self.report.add(self.hypotheses, (), 1e6 + now, now, True)
 
     def _judge(self, t: float, known_at: float) -> list[Event]:
-        """Judge the blocks that are complete in all feet that give samples."""
+        """Judge the blocks that are complete in all feet that give samples, and the newest stride.
+
+        A sample that ends a stride makes the most work in all parts, so this is done at the next one."""
+        self.waits = False
         open_blocks = self._open_blocks
         newest = max(open_blocks)
         complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
         if complete <= self.newest_block:
-            return []
+            return self._report_early(known_at) if self.has_new_cue else []
         followed, self.newest_block = self.newest_block, complete
         empty_blocks = 0
         while self.next_block <= complete - WINDOW_REACH:
@@ -279,23 +288,22 @@ class Activities(ActivityPart):
 
     def _report_early(self, known_at: float) -> list[Event]:
         """Return the events by which what was reported changes with the newest stride."""
-        early = [*self.early]
+        early, self.has_new_cue = [*self.early], False
         if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
             follow(early, self._time(self.stride_cue[0]), self.stride_cue[1:], self._model.chain)
         return self.report.add(self.hypotheses, early[1:], self._time(self.next_block), known_at)
 
-    def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
-        """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
+    def _add_stride(self, stride: StrideTaken, block: int) -> None:
+        """Keep a stride that ends in a block for `flights`, and the cue of its slope."""
         self.walked = True
         self.strides.append(FlightStride.of(stride))
         del self.strides[:-MAX_WAITING_STRIDES]
         length, rise = min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, integrated_rise(stride)))
         self.report.strides.add(stride, length, rise)
         cue = cue_of_stride(slope_evidence(length, rise))
-        if cue is None:
-            return []
-        self.stride_cue = (block, *cue)
-        return self._report_early(stride.known_at)
+        if cue is not None:
+            self.stride_cue = (block, *cue)
+            self.has_new_cue = self.waits = True
 
     def _time(self, index: int) -> float:
         return (self.origin or 0.0) + index * BLOCK_DURATION
@@ -306,6 +314,7 @@ class Activities(ActivityPart):
         self.pressure_height, self.walked = None, False
         self.hypotheses = Hypotheses()
         self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
+        self.has_new_cue = self.waits = False
         self.early = [(NO_ACTIVITY, 1.0)]
 
     def _count_flights(self, t: float, known_at: float) -> list[Event]:
