@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property, lru_cache, partial
+from itertools import repeat
 from math import atan2, dist
 from struct import pack
 
@@ -63,12 +64,11 @@ class Layout:
         if len(self.cells) < 2:
             return ((),) * len(self.cells)
         positions = [*zip(self.xs, self.ys, strict=True)]
-        nearest = sorted([sorted([dist(a, b) for b in positions])[1] for a in positions])  # [0] is the cell itself
+        rows = [[*map(dist, repeat(a), positions)] for a in positions]
+        nearest = sorted([sorted(row)[1] for row in rows])  # [0] is the cell itself
         farthest = NEIGHBOUR_DISTANCE * nearest[len(nearest) // 2]
-        near = [[j for j, b in enumerate(positions) if dist(a, b) <= farthest] for a in positions]
-        return tuple(
-            [tuple(sorted([j for j in js if j != i], key=partial(self.direction, i))) for i, js in enumerate(near)]
-        )
+        near = [[j for j, one in enumerate(row) if one <= farthest and j != i] for i, row in enumerate(rows)]
+        return tuple([tuple(sorted(js, key=partial(self.direction, i))) for i, js in enumerate(near)])
 
     def direction(self, i: int, j: int) -> float:
         """Return the direction from cell `i` to cell `j`, rad from x, -pi to pi."""

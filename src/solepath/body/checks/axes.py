@@ -92,12 +92,13 @@ def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS, eno
         for axis, upper, lower in zip(forces, ends[::2], ends[1::2], strict=True)
         if min(ends) < inf
     ]
-    proper, still = [_close(turns, factor, shares, cut, ups) for factor in (1.0, 0.0)]
+    proper = _close(_turned(turns, 1.0), shares, cut, ups)
+    still = _close([UNTURNED] * len(turns), shares, cut, ups)
     own, unturned = [_residual(ORDERS[0], SIGNS[0], closed) for closed in (proper, still)]
     least = LEAST_RESIDUAL + LEAST_SHARE * unturned
     if own + least <= enough * (unturned + least):
         return [own] + [unturned] * NO_TURN
-    improper, *scaled = [_close(turns, factor, shares, cut, ups) for factor in (-1.0, *SCALES)]
+    improper, *scaled = [_close(_turned(turns, factor), shares, cut, ups) for factor in (-1.0, *SCALES)]
     residuals = [
         _residual(order, signs, proper if (order in ROTATIONS) == (prod(signs) > 0.0) else improper)
         for order in ORDERS
@@ -106,18 +107,23 @@ def closure_residuals(stride: ClosedStride, ends: Sequence[float] = NO_ENDS, eno
     return residuals + [_residual(ORDERS[0], SIGNS[0], closed) for closed in scaled] + [unturned]
 
 
-def _close(
-    vectors: list[Vec3], factor: float, shares: list[list[float]], cut: list[list[float]], ups: list[list[float]]
-) -> tuple[Rows | None, Rows, Rows]:
-    """Return M / T of what is cut off, None without it, and for each end of the stride M / T without gravity, m/s^2.
-
-    `vectors`, rad, times `factor` turn from one middle of an interval to the next, `shares` are the parts that the
-    intervals have in each axis of the mean specific force, m/s^2, `cut` those of 1 m/s^2 more where it is cut off, and
-    `ups` is gravity at both ends."""
+def _turned(vectors: list[Vec3], factor: float) -> list[Turn]:
+    """Return the rotation after each of the vectors, rad, times `factor`."""
     attitude, turns = IDENTITY, []
     for vector in vectors:
         attitude = multiply(attitude, from_rotation_vector(add(ZERO, vector, factor)))
         turns.append(_turn(attitude))
+    return turns
+
+
+def _close(
+    turns: list[Turn], shares: list[list[float]], cut: list[list[float]], ups: list[list[float]]
+) -> tuple[Rows | None, Rows, Rows]:
+    """Return M / T of what is cut off, None without it, and for each end of the stride M / T without gravity, m/s^2.
+
+    `turns` are the rotations in the middle of each interval and at the end, `shares` the parts that the intervals have
+    in each axis of the mean specific force, m/s^2, `cut` those of 1 m/s^2 more where it is cut off, and `ups` is
+    gravity at both ends."""
     columns = [*zip(*turns[:-1], strict=True)]
     sums = _products(columns, shares)
     first, last = [
