@@ -6,14 +6,16 @@ import json
 from functools import cache
 
 from views import fed
+from walks import samples
 
+from solepath import Session
 from solepath.body.activity.activities import Activities
 from solepath.body.activity.foot_blocks import FEATURES, FORCE_FEATURES
 from solepath.body.activity.motion import MOTIONS, load_released_model
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import ActivityChanged, Event
+from solepath.events import ActivityChanged, Event, StrideTaken
 from solepath.foot.cues.gait_cues import GaitCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
@@ -54,6 +56,18 @@ def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
         for sample in walk():
             events += worn.feed(Sample(t=sample.t + t_offset, site=sample.site, acc=sample.acc, gyro=sample.gyro))
     assert "UNKNOWN" in [event.activity.name for event in events if isinstance(event, ActivityChanged)]
+
+
+def test_a_sample_that_ends_a_stride_leaves_activities_to_the_next_sample() -> None:
+    route = Route().stand(3.0).walk(12.0, 1.3).stairs(8).walk(6.0).stand(4.0).walk(8.0, 1.0).stop(3.0)
+    session, has_stride, changes = Session(), set[bool](), 0
+    for sample in samples(route, cells=0):
+        events = session.feed(sample)
+        changed, ended = [any([isinstance(event, kind) for event in events]) for kind in (ActivityChanged, StrideTaken)]
+        assert not (changed and ended)
+        has_stride.add(ended)
+        changes += changed
+    assert has_stride == {True, False} and changes > 10
 
 
 def test_each_feature_has_a_curve_for_each_motion_with_and_without_a_gyroscope() -> None:
