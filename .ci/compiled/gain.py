@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Prints the gain of compiled modules: `python .ci/compiled/gain.py FOLDER`, with the folder that build.py has made.
 
-Processes with the pure and the compiled form take turns, three times; each value is the least processor time of five
-runs in each, so that other work of the machine matters little. The yardstick is that of tests/bench."""
+Processes with the pure and the compiled form take turns, three times; each value is the median processor time of five
+runs in each of them. The yardstick is that of tests/bench."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from statistics import median
 from time import process_time
 from typing import Any
 
@@ -18,8 +19,8 @@ ROOT = Path(__file__).resolve().parents[2]
 TURNS, RUNS = 3, 5
 
 
-def measure() -> dict[str, float]:
-    """Return the microseconds of the yardstick and of each row with the solepath that is imported."""
+def measure() -> dict[str, list[float]]:
+    """Return the microseconds of each run of the yardstick and of each row with the solepath that is imported."""
     sys.path.insert(0, str(ROOT / "tests" / "bench"))
     from measure import no_garbage_collection
     from yardstick import UsualFilter
@@ -41,7 +42,7 @@ def measure() -> dict[str, float]:
     info = [one for one in packets if one.channel == "insole/info"]
     frames = [one for one in packets if one.channel == "insole/frame"]
 
-    def least(items: list[Any], make: Any, before: list[Any]) -> float:
+    def times_of(items: list[Any], make: Any, before: list[Any]) -> list[float]:
         times = []
         for _ in range(RUNS):
             one = make()
@@ -52,31 +53,33 @@ def measure() -> dict[str, float]:
                 for item in items:
                     one.feed(item)
                 times.append((process_time() - started_at) / len(items) * 1e6)
-        return min(times)
+        return times
 
     return {
-        "yardstick": least(samples, UsualFilter, []),
-        "foot sample, inertial": least(samples, Session, []),
-        "foot sample, 96 cells": least(pressure_samples, Session, info),
-        "insole frame, 96 cells: decode": least(frames, lambda: Decoder(Site.LEFT_FOOT), info),
-        "insole frame, 96 cells: session": least(frames, Session, info),
+        "yardstick": times_of(samples, UsualFilter, []),
+        "foot sample, inertial": times_of(samples, Session, []),
+        "foot sample, 96 cells": times_of(pressure_samples, Session, info),
+        "insole frame, 96 cells: decode": times_of(frames, lambda: Decoder(Site.LEFT_FOOT), info),
+        "insole frame, 96 cells: session": times_of(frames, Session, info),
     }
 
 
 def main() -> None:
     """Run the command."""
     forms = {"pure": str(ROOT / "src"), "compiled": str(Path(sys.argv[1]).resolve())}
-    found: dict[str, list[dict[str, float]]] = {form: [] for form in forms}
+    found: dict[str, list[dict[str, list[float]]]] = {form: [] for form in forms}
     for _ in range(TURNS):
         for form, folder in forms.items():
             command = [sys.executable, __file__]
             done = subprocess.run(command, env={**os.environ, "PYTHONPATH": folder}, stdout=subprocess.PIPE, check=True)
             found[form].append(json.loads(done.stdout))
-    best = {form: {row: min([one[row] for one in runs]) for row in runs[0]} for form, runs in found.items()}
+    usual = {
+        form: {row: median(sum([one[row] for one in runs], [])) for row in runs[0]} for form, runs in found.items()
+    }
     print(f"{'':34}{'pure':>10}{'compiled':>12}  ratio to yardstick: pure, compiled")
-    for row in best["pure"]:
-        pure, compiled = (best[form][row] for form in forms)
-        shares = [best[form][row] / best[form]["yardstick"] for form in forms]
+    for row in usual["pure"]:
+        pure, compiled = (usual[form][row] for form in forms)
+        shares = [usual[form][row] / usual[form]["yardstick"] for form in forms]
         print(f"{row:34}{pure:7.1f} us{compiled:9.1f} us{shares[0]:22.3f}{shares[1]:10.3f}")
 
 

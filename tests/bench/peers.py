@@ -4,7 +4,8 @@ In one run on the samples of one foot at 100 Hz it times the yardstick (yardstic
 arithmetic in C, the attitude alone of vqf (as Python and compiled), and all events of solepath, a sample at a time. The
 three forms of the filter end at the same place, or it stops. Needs `pip install vqf` and a C compiler `cc`; a line says
 which is absent. Times are processor times of one thread, medians of five runs after one that is not counted.
-lab/gaitmap_walks.py has the time of gaitmap's whole pipeline, in an environment of its own.
+With `--gaitmap DIR`, gaitmap's whole pipeline is timed too, on both feet of the same walk at once. It runs in an
+environment that lab/gaitmap_walks.py makes in DIR.
 """
 
 from __future__ import annotations
@@ -15,8 +16,11 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ[name] = "1"
 
 import ctypes  # noqa: E402
+import json  # noqa: E402
 import shutil  # noqa: E402
 import subprocess  # noqa: E402
+import sys  # noqa: E402
+from argparse import ArgumentParser  # noqa: E402
 from collections.abc import Callable  # noqa: E402
 from pathlib import Path  # noqa: E402
 from statistics import median  # noqa: E402
@@ -198,16 +202,36 @@ def rows_of(samples: list[Sample], folder: str) -> dict[str, Callable[[], object
     return rows | {"solepath, all events, a sample at a time": lambda: feed_all(Session, samples)}
 
 
+def time_gaitmap(environment: Path, walker: Walker, folder: str) -> float:
+    """Return the median processor time of gaitmap's pipeline on both feet of a walk, us a sample."""
+    sys.path.append(str(Path(__file__).parent / "lab"))
+    from gaitmap_walks import run_in
+
+    path, feet = Path(folder, "feet.npz"), dict[str, Array]()
+    for foot in Foot:
+        samples = walker.samples(foot, RATE, LSM6DSOX)
+        gyro = np.degrees([sample.gyro for sample in samples])
+        feet[foot.value] = np.hstack([[sample.acc for sample in samples], gyro])
+    np.savez(path, rate=RATE, **feet)
+    done = run_in(environment.resolve(), "--time", path, stdout=subprocess.PIPE)
+    return median(json.loads(done.stdout.splitlines()[-1]))
+
+
 def main() -> None:
-    samples: list[Sample] = Walker(ROUTE, seed=1).samples(Foot.LEFT, RATE, LSM6DSOX)
+    parser = ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--gaitmap", type=Path, metavar="DIR", help="time gaitmap too, in an environment there")
+    environment = parser.parse_args().gaitmap
+    walker = Walker(ROUTE, seed=1)
+    samples: list[Sample] = walker.samples(Foot.LEFT, RATE, LSM6DSOX)
     with TemporaryDirectory() as folder:
         rows = rows_of(samples, folder)
         print(f"{machine()}, one used; medians of {RUNS}; {len(samples)} samples of one foot")
-        width, yardstick = max(map(len, rows)), 0.0
-        for name, work in rows.items():
-            _, *times = times_of(work, len(samples), RUNS + 1)
-            yardstick = yardstick or median(times)
-            print(f"{name:{width}}  {median(times):8.2f} us a sample {median(times) / yardstick:8.3f}")
+        found = {name: median(times_of(work, len(samples), RUNS + 1)[1:]) for name, work in rows.items()}
+        if environment:
+            found["gaitmap, whole pipeline, both feet, all at once"] = time_gaitmap(environment, walker, folder)
+    width, (yardstick, *_) = max(map(len, found)), found.values()
+    for name, time in found.items():
+        print(f"{name:{width}}  {time:8.2f} us a sample {time / yardstick:8.3f}")
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ Contacts, and strides by the contact within them, are the same if they are the n
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -35,6 +36,8 @@ VERSION = "2.6.0"
 FEET = ("left", "right")
 ROWS = {"contacts": "initial contact", "toe-offs": "toe-off", "times": "stride time", "lengths": "stride length"}
 """What is compared, and its name in the table."""
+RUNS = 5
+"""Number of runs whose times are printed."""
 NEAR = 0.25
 """Largest distance of two times of the same contact, s."""
 
@@ -137,6 +140,24 @@ def by_gaitmap(rate: float, samples: dict[str, Any], stands: bool) -> dict[str, 
             "lengths": [*zip(one.ic / rate, space.parameters_[key].stride_length.reindex(one.index), strict=True)],
         }  # fmt: skip
     return found
+
+
+def time_pipeline(path: Path) -> None:
+    """Print the processor times of gaitmap's pipeline on the samples of both feet in a file, us a sample, as JSON.
+
+    The file of numpy has the rate, Hz, and for each foot rows of specific force, m/s^2, and angular rate, degrees/s."""
+    import numpy as np
+    import pandas as pd
+
+    columns = [f"{sensor}_{axis}" for sensor in ("acc", "gyr") for axis in "xyz"]
+    data, times = np.load(path), []
+    samples = {foot: pd.DataFrame(data[foot], columns=columns) for foot in FEET}
+    for _ in range(RUNS + 1):  # in the first run, numba compiles
+        started_at = process_time()
+        found = by_gaitmap(float(data["rate"]), samples, stands=True)
+        times.append((process_time() - started_at) / sum(map(len, samples.values())) * 1e6)
+    assert all([found[foot]["lengths"] for foot in FEET]), "gaitmap found no strides"
+    print(json.dumps(times[1:]))
 
 
 def by_solepath(rate: float, samples: dict[str, Any], together: bool) -> tuple[dict[str, Any], float, list[str]]:
@@ -243,21 +264,29 @@ def compare() -> None:
     print("\n" + "\n".join(costs))
 
 
+def run_in(folder: Path, *arguments: object, **options: Any) -> subprocess.CompletedProcess[str]:
+    """Run this script with arguments in the environment in a folder, on one processor."""
+    threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")}
+    command = [prepare(folder), Path(__file__).resolve(), "--environment", folder, *map(str, arguments)]
+    paths = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    return subprocess.run(command, env=paths | threads, text=True, check=False, **options)
+
+
 def main() -> None:
     parser = ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     place = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "solepath" / f"gaitmap-{VERSION}"
     parser.add_argument(
         "--environment", type=Path, default=place, help="folder of the environment (default: %(default)s)"
     )
-    folder = parser.parse_args().environment.resolve()
-    if Path(sys.prefix).resolve() == folder and find_spec("gaitmap"):
+    parser.add_argument("--time", type=Path, metavar="FILE", help="only time gaitmap, on the samples of a .npz file")
+    arguments = parser.parse_args()
+    folder = arguments.environment.resolve()
+    if not (Path(sys.prefix).resolve() == folder and find_spec("gaitmap")):
+        sys.exit(run_in(folder, *(["--time", arguments.time] if arguments.time else [])).returncode)
+    if arguments.time:
+        time_pipeline(arguments.time)
+    else:
         compare()
-        return
-    python = prepare(folder)
-    paths = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
-    threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")}
-    command = [python, Path(__file__).resolve(), "--environment", folder]
-    sys.exit(subprocess.run(command, env=paths | threads, check=False).returncode)
 
 
 if __name__ == "__main__":
