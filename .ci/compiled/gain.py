@@ -25,6 +25,7 @@ def measure() -> dict[str, list[float]]:
     from measure import no_garbage_collection
     from yardstick import UsualFilter
 
+    from bench import time_packets
     from solepath import Foot, Session, Site
     from solepath.emulate.radio import CLEAN
     from solepath.emulate.routes.route import Route
@@ -38,7 +39,8 @@ def measure() -> dict[str, list[float]]:
     walker = Walker(route, seed=1)
     samples = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
     pressure_samples = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT))
-    packets = [one for one in emulate(route, radio=CLEAN, seed=1).packets if one.site is Site.LEFT_FOOT]
+    walk = emulate(route, radio=CLEAN, seed=1).packets
+    packets = [one for one in walk if one.site is Site.LEFT_FOOT]
     info = [one for one in packets if one.channel == "insole/info"]
     frames = [one for one in packets if one.channel == "insole/frame"]
 
@@ -61,6 +63,7 @@ def measure() -> dict[str, list[float]]:
         "foot sample, 96 cells": times_of(pressure_samples, Session, info),
         "insole frame, 96 cells: decode": times_of(frames, lambda: Decoder(Site.LEFT_FOOT), info),
         "insole frame, 96 cells: session": times_of(frames, Session, info),
+        "a stride's last frame, the longest": [time_packets(walk)[1][-1]],
     }
 
 
