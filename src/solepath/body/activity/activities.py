@@ -77,10 +77,8 @@ class Activities(ActivityPart):
     """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
     stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
-    has_new_cue: bool = False
-    """Flag: that cue was not in a report yet."""
     waits: bool = False
-    """Flag: a block has ended or a stride has a new cue, and neither was judged yet."""
+    """Flag: a block is complete or a stride has a cue, and it was not judged yet."""
     flights: Flights = state(factory=Flights)
     held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
@@ -147,7 +145,7 @@ class Activities(ActivityPart):
                     side.close()
                     self.report.strides.tracked = self.report.strides.tracked or side.tracked
                     side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
-                    self.waits = True
+                    self.waits = self.waits or self._newest_complete > self.newest_block
                 if self.waits and not any([isinstance(event, StrideTaken) for event in events]):
                     outputs += self._judge(t, view.known_at)
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None)
@@ -193,6 +191,13 @@ class Activities(ActivityPart):
         """Numbers of the blocks under way, of the feet that give samples."""
         return [side.index for side in self.feet.values() if side.index is not None]
 
+    @property
+    def _newest_complete(self) -> int:
+        """Number of the newest block that is complete in all feet that give samples."""
+        open_blocks = self._open_blocks
+        newest = max(open_blocks)
+        return min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
+
     def finish(self, now: float) -> Outputs:
         """Return the final activities, including the last second, because no more samples come."""
         if self.held:
@@ -209,12 +214,9 @@ class Activities(ActivityPart):
         """Judge the blocks that are complete in all feet that give samples, and the newest stride.
 
         A sample that ends a stride makes the most work in all parts, so this is done at the next one."""
-        self.waits = False
-        open_blocks = self._open_blocks
-        newest = max(open_blocks)
-        complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
+        self.waits, complete = False, self._newest_complete
         if complete <= self.newest_block:
-            return self._report_early(known_at) if self.has_new_cue else []
+            return self._report_early(known_at)
         followed, self.newest_block = self.newest_block, complete
         empty_blocks = 0
         while self.next_block <= complete - WINDOW_REACH:
@@ -288,7 +290,7 @@ class Activities(ActivityPart):
 
     def _report_early(self, known_at: float) -> list[Event]:
         """Return the events by which what was reported changes with the newest stride."""
-        early, self.has_new_cue = [*self.early], False
+        early = [*self.early]
         if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
             follow(early, self._time(self.stride_cue[0]), self.stride_cue[1:], self._model.chain)
         return self.report.add(self.hypotheses, early[1:], self._time(self.next_block), known_at)
@@ -302,8 +304,7 @@ class Activities(ActivityPart):
         self.report.strides.add(stride, length, rise)
         cue = cue_of_stride(slope_evidence(length, rise))
         if cue is not None:
-            self.stride_cue = (block, *cue)
-            self.has_new_cue = self.waits = True
+            self.stride_cue, self.waits = (block, *cue), True
 
     def _time(self, index: int) -> float:
         return (self.origin or 0.0) + index * BLOCK_DURATION
@@ -314,7 +315,7 @@ class Activities(ActivityPart):
         self.pressure_height, self.walked = None, False
         self.hypotheses = Hypotheses()
         self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
-        self.has_new_cue = self.waits = False
+        self.waits = False
         self.early = [(NO_ACTIVITY, 1.0)]
 
     def _count_flights(self, t: float, known_at: float) -> list[Event]:
