@@ -31,7 +31,7 @@ LOOK_EVERY = 61
 
 STAYS = """
 Activities._restart: feet flights strides
-Activities.reset: feet* held* apart flights.reset() left.feet.restart() right.feet.restart()
+Activities.reset: feet* flights* held* apart flights.reset() left.feet.restart() right.feet.restart()
 AirPressure.reset: degraded apart
 Altitude.reset: base* noise now*
 AnglePerMetre.reset: activity limitation_reported apart flights.reset()

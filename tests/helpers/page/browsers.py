@@ -9,7 +9,7 @@ import asyncio
 import re
 import shutil
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from contextlib import asynccontextmanager, contextmanager, suppress
 from typing import Any, TypeVar
 
 from attrs import define, field
@@ -164,5 +164,8 @@ async def window(
         tab.on("websocket", lambda socket: view.requests.append(socket.url))
         await tab.goto(url)
         yield view
-    finally:
-        await context.close()
+    except BaseException:
+        with suppress(Exception):  # a browser that has died cannot close it, and is not what went wrong
+            await context.close()
+        raise
+    await context.close()

@@ -107,7 +107,7 @@ async def _of_a_walk(view: Window, radio: WebBluetooth, bench: Bench, url: str) 
     radio.silent = False
     await radio.choose(right)
     bench.walk_from(asyncio.get_running_loop().time())
-    await view.until(STRIDES.format(6), patience=PATIENCE)
+    await view.until(STRIDES.format(6), patience=3.0 * PATIENCE)  # the walk takes 50 s, and what is late waits
     yield "walking"
     radio.reachable = False
     await radio.lose(left)

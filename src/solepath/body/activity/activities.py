@@ -141,12 +141,13 @@ class Activities(ActivityPart):
                 air = self.pressure_height or self._make_pressure_height()
                 air.add(view.foot, floor(block_number), sample.air_pressure)
             if acc is not None:
+                has_waited = self.waits
                 if side.index is None or block_number >= side.index + 1:
                     side.close()
                     self.report.strides.tracked = self.report.strides.tracked or side.tracked
                     side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
                     self.waits = self.waits or self._newest_complete > self.newest_block
-                if self.waits and not any([isinstance(event, StrideTaken) for event in events]):
+                if has_waited or self.waits and not any([isinstance(event, StrideTaken) for event in events]):
                     outputs += self._judge(t, view.known_at)
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None)
             if events:
@@ -213,7 +214,7 @@ class Activities(ActivityPart):
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples, and the newest stride.
 
-        A sample that ends a stride makes the most work in all parts, so this is done at the next one."""
+        A sample that ends a stride makes the most work in all parts, so this is done at the next sample."""
         self.waits, complete = False, self._newest_complete
         if complete <= self.newest_block:
             return self._report_early(known_at)
