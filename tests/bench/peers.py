@@ -4,8 +4,8 @@ In one run on the samples of one foot at 100 Hz it times the yardstick (yardstic
 arithmetic in C, the attitude alone of vqf (as Python and compiled), and all events of solepath, a sample at a time. The
 three forms of the filter end at the same place, or it stops. Needs `pip install vqf` and a C compiler `cc`; a line says
 which is absent. Times are processor times of one thread, medians of five runs after one that is not counted.
-With `--gaitmap DIR`, gaitmap's whole pipeline is timed too, on both feet of the same walk at once. It runs in an
-environment that lab/gaitmap_walks.py makes in DIR.
+With `--gaitmap DIR`, gaitmap's whole pipeline is timed too, on the same samples at once. It runs in an environment
+that lab/gaitmap_walks.py makes in DIR.
 """
 
 from __future__ import annotations
@@ -198,21 +198,18 @@ def rows_of(samples: list[Sample], folder: str) -> dict[str, Callable[[], object
     try:
         rows |= attitudes(samples)
     except ImportError:
-        print("vqf is not installed")
+        print("vqf is not installed: pip install vqf")
     return rows | {"solepath, all events, a sample at a time": lambda: feed_all(Session, samples)}
 
 
-def time_gaitmap(environment: Path, walker: Walker, folder: str) -> float:
-    """Return the median processor time of gaitmap's pipeline on both feet of a walk, us a sample."""
+def time_gaitmap(environment: Path, samples: list[Sample], folder: str) -> float:
+    """Return the median processor time of gaitmap's pipeline on the samples of a left foot, us a sample."""
     sys.path.append(str(Path(__file__).parent / "lab"))
     from gaitmap_walks import run_in
 
-    path, feet = Path(folder, "feet.npz"), dict[str, Array]()
-    for foot in Foot:
-        samples = walker.samples(foot, RATE, LSM6DSOX)
-        gyro = np.degrees([sample.gyro for sample in samples])
-        feet[foot.value] = np.hstack([[sample.acc for sample in samples], gyro])
-    np.savez(path, rate=RATE, **feet)
+    path = Path(folder, "foot.npz")
+    gyro = np.degrees([sample.gyro for sample in samples])
+    np.savez(path, rate=RATE, left=np.hstack([[sample.acc for sample in samples], gyro]))
     done = run_in(environment.resolve(), "--time", path, stdout=subprocess.PIPE)
     return median(json.loads(done.stdout.splitlines()[-1]))
 
@@ -221,14 +218,15 @@ def main() -> None:
     parser = ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--gaitmap", type=Path, metavar="DIR", help="time gaitmap too, in an environment there")
     environment = parser.parse_args().gaitmap
-    walker = Walker(ROUTE, seed=1)
-    samples: list[Sample] = walker.samples(Foot.LEFT, RATE, LSM6DSOX)
+    samples: list[Sample] = Walker(ROUTE, seed=1).samples(Foot.LEFT, RATE, LSM6DSOX)
     with TemporaryDirectory() as folder:
         rows = rows_of(samples, folder)
         print(f"{machine()}, one used; medians of {RUNS}; {len(samples)} samples of one foot")
         found = {name: median(times_of(work, len(samples), RUNS + 1)[1:]) for name, work in rows.items()}
         if environment:
-            found["gaitmap, whole pipeline, both feet, all at once"] = time_gaitmap(environment, walker, folder)
+            found["gaitmap, whole pipeline, all at once"] = time_gaitmap(environment, samples, folder)
+        else:
+            print("no gaitmap: --gaitmap DIR makes an environment there, with pip install gaitmap gaitmap_mad")
     width, (yardstick, *_) = max(map(len, found)), found.values()
     for name, time in found.items():
         print(f"{name:{width}}  {time:8.2f} us a sample {time / yardstick:8.3f}")
