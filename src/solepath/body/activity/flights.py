@@ -83,9 +83,7 @@ class FlightStride(NamedTuple):
     @classmethod
     def of(cls, stride: StrideTaken) -> FlightStride:
         """Return what flights need of `stride`."""
-        return cls(
-            stride.foot, stride.t_start, stride.t_end, stride.height_change, stride.known_at, bool(stride.flaws)
-        )
+        return cls(stride.foot, stride.t_start, stride.t_end, stride.height_change, stride.known_at, bool(stride.flaws))
 
 
 @define
