@@ -111,6 +111,13 @@ def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_d
     assert [found.at(t) for t in (3.0, 7.0, 11.0, 15.0, 20.0)] == [STILL, activity, activity, activity, STILL]
 
 
+@pytest.mark.parametrize("up", [True, False])
+def test_a_lift_that_sets_off_as_the_recording_begins_goes_where_its_last_pulse_says(up):
+    sign = 1.0 if up else -1.0
+    events = events_of(samples(lambda t: ride_acceleration(t + 0.2, 0.0, 16.0, sign), 24.0))
+    assert [event.up for event in events if isinstance(event, LiftRidden)] == [up]
+
+
 def width_one_model():
     """Return a model of three states with equal covariances, whose means of the log variance differ by 1."""
 

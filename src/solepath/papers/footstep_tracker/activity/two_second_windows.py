@@ -222,6 +222,9 @@ class TwoSecondWindows(ActivityPart):
                 if index - ride.index <= LONGEST_PULSE:
                     return []
                 self.standing |= {foot: StandingForce(window.mean, QUICK_SHARE) for foot, window in windows.items()}
+                if ride.index <= LONGEST_PULSE:  # the first standing was the pulse of a lift, and this is standing
+                    ride.up, ride.index = not ride.up, index
+                    return []
                 pulse = 0
             elif pulse == 0 and not ride.braking and index - ride.index <= LONGEST_RIDE:
                 return []
