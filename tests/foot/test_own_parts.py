@@ -158,6 +158,8 @@ def test_doubles_come_back_as_they_were_and_other_arrays_are_refused_before_thei
     assert loaded == one and loaded.by_cell.typecode == "d"
     with pytest.raises(TypeError, match=r"Counts\.counts: <class 'array.array'> is no .*Doubles"):
         save(Counts(array("q", [2**62 + 1])))
+    with pytest.raises(TypeError, match="is no Doubles"):
+        save(Sums(Doubles(array("q", [2**62 + 1]))))
     with pytest.raises(TypeError, match=r"Rows\.rows: only bytes and Doubles have a row size"):
         save(Rows())
 

@@ -149,7 +149,7 @@ class RowNode:
     """Number of items in each row, of which `Doubles` hold a whole number."""
 
     def save(self, value: Any) -> Json:
-        items = [self.of.save(item) for item in value]
+        items = [self.of.save(item) for item in self._checked(value)]
         max_length = getattr(value, "maxlen", None)
         return items if max_length is None else {"maxlen": max_length, "is": items}
 
@@ -162,7 +162,7 @@ class RowNode:
     def write(self, value: Any, lists: Lists) -> None:
         if self.kind is deque:
             _LIMIT.write(value.maxlen, lists)
-        lists.ints.append(len(value))
+        lists.ints.append(len(self._checked(value)))
         if isinstance(self.of, NumberNode):
             lists[self.of.stream].extend(value)
         else:
@@ -181,6 +181,12 @@ class RowNode:
         if len(numbers) != count:
             raise SnapshotError("it was cut short")
         return self._row(numbers, max_length)
+
+    def _checked(self, value: Any) -> Any:
+        """Return the value; raise TypeError for an array of another typecode, whose values would change."""
+        if self.kind is Doubles and value.typecode != "d":
+            raise TypeError(f"{value!r} is no Doubles")
+        return value
 
     def _row(self, items: list[Any], max_length: int | None) -> Any:
         if max_length is not None and max_length < len(items):

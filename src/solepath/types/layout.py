@@ -64,10 +64,12 @@ class Layout:
         if len(self.cells) < 2:
             return ((),) * len(self.cells)
         positions = [*zip(self.xs, self.ys, strict=True)]
-        rows = [[*map(dist, repeat(a), positions)] for a in positions]
-        nearest = sorted([sorted(row)[1] for row in rows])  # [0] is the cell itself
+        nearest = sorted([sorted(map(dist, repeat(a), positions))[1] for a in positions])  # [0] is the cell itself
         farthest = NEIGHBOUR_DISTANCE * nearest[len(nearest) // 2]
-        near = [[j for j, one in enumerate(row) if one <= farthest and j != i] for i, row in enumerate(rows)]
+        near = [
+            [j for j, one in enumerate(map(dist, repeat(a), positions)) if one <= farthest and j != i]
+            for i, a in enumerate(positions)
+        ]
         return tuple([tuple(sorted(js, key=partial(self.direction, i))) for i, js in enumerate(near)])
 
     def direction(self, i: int, j: int) -> float:

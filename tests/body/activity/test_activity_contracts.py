@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 from functools import cache
 
+import pytest
+from attrs import evolve
 from views import fed
-from walks import samples
+from walks import of, samples
 
 from solepath import Session
 from solepath.body.activity.activities import Activities
@@ -58,16 +60,50 @@ def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
     assert "UNKNOWN" in [event.activity.name for event in events if isinstance(event, ActivityChanged)]
 
 
+ROUTE = Route().stand(3.0).walk(12.0, 1.3).stairs(8).walk(6.0).stand(4.0).walk(8.0, 1.0).jog(12.0).stop(3.0)
+
+
 def test_a_sample_that_ends_a_stride_leaves_activities_to_the_next_sample() -> None:
-    route = Route().stand(3.0).walk(12.0, 1.3).stairs(8).walk(6.0).stand(4.0).walk(8.0, 1.0).stop(3.0)
     session, has_stride, changes = Session(), set[bool](), 0
-    for sample in samples(route, cells=0):
+    for sample in samples(ROUTE, cells=0):
         events = session.feed(sample)
         changed, ended = [any([isinstance(event, kind) for event in events]) for kind in (ActivityChanged, StrideTaken)]
         assert not (changed and ended)
         has_stride.add(ended)
         changes += changed
     assert has_stride == {True, False} and changes > 10
+
+
+@pytest.mark.parametrize("rate", [25.0, 100.0])
+def test_no_activity_begins_after_the_sample_that_shows_it(rate: float) -> None:
+    session, changes = Session(), 0
+    for sample in [one for one in samples(ROUTE, cells=0, rate=rate) if one.site is Site.LEFT_FOOT]:
+        changed = of(ActivityChanged, session.feed(sample))
+        assert all([event.t <= sample.t and event.known_at <= sample.known_at for event in changed]), changed
+        changes += len(changed)
+    assert changes > 10
+
+
+def test_no_activity_is_known_before_the_stride_that_shows_it() -> None:
+    session, changes, stride_known_at = Session(), 0, 0.0
+    for sample in samples(ROUTE, cells=0):
+        late = 0.4 if sample.site is Site.LEFT_FOOT else 0.0
+        events = session.feed(evolve(sample, known_at=sample.t + late))
+        changed = [event for event in of(ActivityChanged, events) if not event.final]
+        assert all([event.known_at >= stride_known_at for event in changed]), changed
+        changes += stride_known_at > sample.known_at and bool(changed)
+        stride_known_at = max([event.known_at for event in of(StrideTaken, events)], default=0.0)
+    assert changes > 0
+
+
+def test_strides_in_every_sample_do_not_keep_activities_from_being_judged() -> None:
+    worn, (taken, *_) = WornPart(), of(StrideTaken, Session().feed(samples(ROUTE, cells=0)))
+    found, sizes = list[Event](), list[int]()
+    for sample in walk():
+        stride = evolve(taken, t=sample.t, known_at=sample.t, t_start=sample.t - 0.1, t_end=sample.t)
+        found += fed(worn.part, worn.feet[Foot.LEFT], evolve(sample, site=Site.LEFT_FOOT), [stride])
+        sizes.append(len(worn.saved()))
+    assert of(ActivityChanged, found) and max(sizes) < 2.0 * sizes[len(sizes) // 2]
 
 
 def test_each_feature_has_a_curve_for_each_motion_with_and_without_a_gyroscope() -> None:

@@ -6,10 +6,10 @@ both feet's motion, the force that an elevator adds on a standing foot (elevator
 pressure, if there is a barometer (pressure_height.py). Viterbi's algorithm finds the sequence (hypotheses.py).
 
 Latency: a block enters the sequence when two more blocks have come, 1 to 1.5 s after it. Until then a state machine
-(early.py) reports what the newest blocks show, up to half a second after it happens, and each stride at its end. All of
-that is not final. The segments on which all likely sequences agree are reported again as final, mostly seconds later.
-Standing may turn out to be a ride whose start was not detected, so it becomes final after up to a minute; the end of a
-ride becomes final after 12 s."""
+(early.py) reports what the newest blocks show, up to half a second after it happens, and each stride at the sample
+after its end, unless its block is judged then. All of that is not final. The segments on which all likely sequences
+agree are reported again as final, mostly seconds later. Standing may turn out to be a ride whose start was not
+detected, so it becomes final after up to a minute; the end of a ride becomes final after 12 s."""
 
 from __future__ import annotations
 
@@ -77,8 +77,8 @@ class Activities(ActivityPart):
     """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
     stride_cue: tuple[int, ActivityCue, float] | None = None
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
-    waits: bool = False
-    """Flag: a block is complete or a stride has a cue, and it was not judged yet."""
+    waits: float | None = None
+    """Time at which a complete block or a stride's cue was known that is not judged yet, s; None if none waits."""
     flights: Flights = state(factory=Flights)
     held: list[ActivityChanged | Ride] = state(factory=list)
     """Last activities before a reset of all feet, and that nothing is known from then on, until something is fed."""
@@ -141,14 +141,15 @@ class Activities(ActivityPart):
                 air = self.pressure_height or self._make_pressure_height()
                 air.add(view.foot, floor(block_number), sample.air_pressure)
             if acc is not None:
-                has_waited = self.waits
+                has_waited = self.waits is not None
                 if side.index is None or block_number >= side.index + 1:
                     side.close()
                     self.report.strides.tracked = self.report.strides.tracked or side.tracked
                     side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
-                    self.waits = self.waits or self._newest_complete > self.newest_block
-                if has_waited or self.waits and not any([isinstance(event, StrideTaken) for event in events]):
-                    outputs += self._judge(t, view.known_at)
+                    if self.waits is None and self._newest_complete > self.newest_block:
+                        self.waits = view.known_at
+                if self.waits is not None and (has_waited or not any([isinstance(one, StrideTaken) for one in events])):
+                    outputs += self._judge(t, max(view.known_at, self.waits))
                 side.add(acc, sample.gyro, view.velocity if view.levelled else None)
             if events:
                 side.add_events(events, view.position[2])
@@ -214,8 +215,9 @@ class Activities(ActivityPart):
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples, and the newest stride.
 
-        A sample that ends a stride makes the most work in all parts, so this is done at the next sample."""
-        self.waits, complete = False, self._newest_complete
+        A sample that ends a stride makes the most work in all parts, so what it completes waits for the next sample,
+        whatever that ends."""
+        self.waits, complete = None, self._newest_complete
         if complete <= self.newest_block:
             return self._report_early(known_at)
         followed, self.newest_block = self.newest_block, complete
@@ -305,7 +307,7 @@ class Activities(ActivityPart):
         self.report.strides.add(stride, length, rise)
         cue = cue_of_stride(slope_evidence(length, rise))
         if cue is not None:
-            self.stride_cue, self.waits = (block, *cue), True
+            self.stride_cue, self.waits = (block, *cue), stride.known_at
 
     def _time(self, index: int) -> float:
         return (self.origin or 0.0) + index * BLOCK_DURATION
@@ -316,7 +318,7 @@ class Activities(ActivityPart):
         self.pressure_height, self.walked = None, False
         self.hypotheses = Hypotheses()
         self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
-        self.waits = False
+        self.waits = None
         self.early = [(NO_ACTIVITY, 1.0)]
 
     def _count_flights(self, t: float, known_at: float) -> list[Event]:
@@ -331,5 +333,5 @@ class Activities(ActivityPart):
             if activity not in GAITS:
                 activity = self.report.strides.gait(stride.t_start, stride.t_end)
             direction = STAIR_DIRECTIONS.get(activity, 0)
-            events += self.flights.add_stride(stride, direction, max(known_at, stride.known_at))
+            events += self.flights.add_stride(stride, direction, known_at)
         return events + self.flights.advance(t, known_at)

@@ -3,7 +3,7 @@
 `Flights` works with any method that judges single strides (1 upstairs, -1 downstairs, 0 level, None: not known):
 
     flights = Flights()
-    for each StrideTaken of either foot:  events += flights.add_stride(FlightStride.of(stride), direction, known_at)
+    for each StrideTaken of either foot:  events += flights.add_stride(FlightStride.of(stride), direction, judged_at)
     now and then, with the time:          events += flights.advance(t, known_at)
 
 A flight ends after as many consecutive level strides as there are feet with sensors: a landing gives each foot at least
@@ -131,10 +131,11 @@ class Flights:
         """Discard the flight under way, because the clock restarts or another device is worn."""
         self.direction, self.feet = 0, per_foot(FootClimb)
 
-    def add_stride(self, stride: FlightStride, direction: int | None, known_at: float) -> list[FlightClimbed]:
-        """Add a stride of either foot that is known at `known_at`, s, and return the flights that it ends.
+    def add_stride(self, stride: FlightStride, direction: int | None, judged_at: float) -> list[FlightClimbed]:
+        """Add a stride of either foot that is judged at `judged_at`, s, and return the flights that it ends.
 
         `direction` is 1 upstairs, -1 downstairs, 0 level, None when it could not be judged."""
+        known_at = max(judged_at, stride.known_at)
         foot, height = self.feet[stride.foot], stride.height_change
         trusted = direction is not None and is_stair_rise(height, stride.is_flawed)
         events: list[FlightClimbed] = []
