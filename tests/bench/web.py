@@ -13,7 +13,7 @@ from time import monotonic
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers" / folder) for folder in ("", "page")]
 
 from browsers import Browser  # noqa: E402
-from web_pages import PATIENCE, measure_site, open_site, ready  # noqa: E402
+from web_pages import measure_site, open_site, ready  # noqa: E402
 
 from solepath.cli.web import size_table  # noqa: E402
 from solepath.emulate import emulate  # noqa: E402
@@ -40,7 +40,7 @@ async def measure(chromium: Browser, folder: Path) -> None:
         started = monotonic()
         async with open_site(chromium, url, still=False) as view:
             print(f"first start: {monotonic() - started:.1f} s")
-            await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
+            await view.until("navigator.serviceWorker.controller !== null")
             started = monotonic()
             await view.tab.reload()
             await ready(view)
@@ -52,7 +52,7 @@ async def measure(chromium: Browser, folder: Path) -> None:
                 await ready(view)
                 print(f"start without the server: {monotonic() - started:.1f} s")
             await view.tab.locator("#demo").click()
-            await view.until("solepath.state.playback !== null", patience=PATIENCE)
+            await view.until("solepath.state.playback !== null")
             seconds = await view.tab.evaluate(COMPUTE)
             length = await view.tab.evaluate("solepath.state.playback.end - solepath.state.playback.begin")
             print(f"the demonstration of {length:.0f} s computed in {seconds:.1f} s, drawn meanwhile")

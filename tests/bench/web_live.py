@@ -29,7 +29,7 @@ from attrs import frozen  # noqa: E402
 from browsers import Browser, Window, browsing, program, why_not, window  # noqa: E402
 from measure import machine  # noqa: E402
 from scripted_sensors import connect  # noqa: E402
-from web_pages import PATIENCE, ready  # noqa: E402
+from web_pages import ready  # noqa: E402
 from yardstick import UsualFilter  # noqa: E402
 
 from bench import time_each  # noqa: E402
@@ -149,7 +149,7 @@ async def first_screen(view: Window, load: Any) -> float:
     """Return the time after which a person can choose a sensor, s; wait until all is ready."""
     started_at = monotonic()
     await load
-    await view.until(USABLE, patience=PATIENCE)
+    await view.until(USABLE)
     usable = monotonic() - started_at
     await ready(view)
     return usable
@@ -163,7 +163,7 @@ async def time_starts(chromium: Browser, folder: Path) -> None:
             url = server.enter_context(serving(folder))
             async with window(chromium, "about:blank", **PHONE) as view:
                 cold.append(await first_screen(view, view.tab.goto(url)))
-                await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
+                await view.until("navigator.serviceWorker.controller !== null")
                 server.close()
                 await view.tab.reload()
                 await ready(view)
@@ -185,7 +185,7 @@ async def walk(chromium: Browser, folder: Path, seconds: float) -> None:
             await connect(view, [packet for packet in packets if packet.channel not in INSOLE.streams], INSOLE)
             await view.tab.evaluate("source.postMessage(null)")
             await worker.evaluate(STAMP.replace("TIMED", f"`{TIMED}`"), [url, await view.tab.evaluate(BEGAN)])
-            await view.until(WALKING, patience=PATIENCE)
+            await view.until(WALKING)
             await asyncio.sleep(SETTLING)
             early = (*await view.memory(), await resident(chromium))
             process = await page_process(chromium)

@@ -14,7 +14,6 @@ from browsers import Browser, window
 from here import EXAMPLES, ROOT
 from recordings import recorded
 from walks import insoles
-from web_pages import PATIENCE
 
 from solepath.show.web.pyodide import BuildError, package_files
 from solepath.show.web.serve import serving
@@ -56,9 +55,9 @@ async def test_a_recording_is_played_and_every_stride_shown(chromium: Browser, f
     recorded(tmp_path / "walk.jsonl", WALK.packets)
     with serving(folder) as url:
         async with window(chromium, url) as view:
-            await view.until(READY, patience=PATIENCE)
+            await view.until(READY)
             await view.tab.locator("#file").set_input_files(tmp_path / "walk.jsonl")
-            await view.until("document.getElementById('out').textContent.includes('has ended')", patience=PATIENCE)
+            await view.until("document.getElementById('out').textContent.includes('has ended')")
             assert (await view.text("out")).count(" m\n") == strides()
             assert (await view.text("out")).count("right  EveryHeelStrike") >= 1
             assert not [one for one in view.requests if not one.startswith(url)]

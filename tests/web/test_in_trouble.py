@@ -9,7 +9,7 @@ import pytest
 from browsers import Browser, Window, window
 from here import PROTOCOL
 from scripted_sensors import STREAM, WALK, connect
-from web_pages import PATIENCE, READY, WORDS, open_site, ready
+from web_pages import READY, WORDS, open_site, ready
 
 from solepath.recording import read_packets
 from solepath.show.web.serve import serving
@@ -65,7 +65,7 @@ async def restart(view: Window) -> None:
     await view.tab.evaluate("computer.kill()")
     await view.until("document.getElementById('offline').innerText.includes('has stopped')")
     await view.tab.locator("#retry").click()
-    await view.until(READY, patience=PATIENCE)
+    await view.until(READY)
 
 
 @pytest.mark.long

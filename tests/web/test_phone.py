@@ -13,7 +13,7 @@ from browsers import Browser, Window
 from plain_tabs import OPEN_FILE, plain_tab
 from plan_files import format_floorplan
 from scripted_sensors import WALK_AT_ONCE, connect
-from web_pages import PATIENCE, WORDS, open_site, ready
+from web_pages import WORDS, open_site, ready
 
 from solepath.emulate.routes.ways import BuildingWalk, case_study
 from solepath.emulate.walk import EmulatedWalk
@@ -62,7 +62,7 @@ async def go_on(view: Any, until: float) -> None:
 
 async def shown(view: Window, t: float) -> Any:
     """Return what the page shows once it shows this time, s."""
-    await view.until(f"solepath.state.t >= {t - 0.5}", patience=PATIENCE)
+    await view.until(f"solepath.state.t >= {t - 0.5}")
     return await view.tab.evaluate(STATE)
 
 
@@ -139,7 +139,7 @@ async def test_a_walk_goes_on_while_the_page_is_hidden_and_after_it_was_frozen(
             await view.until(f"document.getElementById('choose-recipe').value === '{RECIPE}'")
             await connect(view, walk()[1].packets, PROFILE_20HZ)
             await go_on(view, LOST)
-            await view.until(f"solepath.state.t >= {LOST - 0.5}", patience=PATIENCE)
+            await view.until(f"solepath.state.t >= {LOST - 0.5}")
             await view.hide()
             drawn = await view.evaluate("solepath.messages")
             await go_on(view, NARROWED)
@@ -153,7 +153,7 @@ async def test_a_walk_goes_on_while_the_page_is_hidden_and_after_it_was_frozen(
             await asyncio.sleep(1.0)
             assert await view.evaluate("solepath.state.t") < NARROWED + 1.0
             await view.show()
-            await view.until(f"solepath.state.t >= {LATE - 0.5} && solepath.state.place.decided", patience=PATIENCE)
+            await view.until(f"solepath.state.t >= {LATE - 0.5} && solepath.state.place.decided")
             await view.evaluate("document.getElementById('end').click()")
             await view.until("document.querySelectorAll('#walks li').length === 1")
             assert recorded(await view.evaluate(RECORDED)) == sent(LATE)

@@ -11,7 +11,7 @@ from urllib.request import urlopen
 
 import pytest
 from browsers import Browser, Window
-from web_pages import PATIENCE, WORDS, demo_packets, open_site, ready, scene_of
+from web_pages import WORDS, demo_packets, open_site, ready, scene_of
 
 from solepath.show.page.messages import encode
 from solepath.show.web.serve import serving
@@ -28,7 +28,7 @@ async def test_without_its_server_the_demonstration_gives_the_strides_that_cpyth
     with ExitStack() as server:
         url = server.enter_context(serving(site))
         async with open_site(chromium, url) as view:
-            await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
+            await view.until("navigator.serviceWorker.controller !== null")
             server.close()
             with pytest.raises(URLError):
                 urlopen(url)
@@ -38,14 +38,14 @@ async def test_without_its_server_the_demonstration_gives_the_strides_that_cpyth
             await view.until("solepath.state.playback?.state === 'playing' && solepath.frames > 10")
             await view.until("solepath.state.feet.left?.cells?.length === 96")
             await view.tab.evaluate(TO_THE_END)
-            await view.until("solepath.state.playback.state === 'ended'", patience=PATIENCE)
+            await view.until("solepath.state.playback.state === 'ended'")
             shown = await view.tab.evaluate("({ feet: solepath.state.feet, tracks: solepath.state.tracks })")
             for foot in ("left", "right"):
                 assert shown["feet"][foot]["strides"] == expected["frame"]["feet"][foot]["strides"] >= 4
                 assert shown["feet"][foot]["distance"] == expected["frame"]["feet"][foot]["distance"]
                 assert shown["tracks"][foot] == expected["tracks"][foot]
             await view.tab.locator("#report").click()
-            await view.until("!document.getElementById('report-file').hidden", patience=PATIENCE)
+            await view.until("!document.getElementById('report-file').hidden")
             async with view.tab.context.expect_page() as opening:
                 await view.tab.locator("#report-link").click()
             report = await opening.value

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from browsers import Browser, Window
 from web_bluetooth import web_bluetooth
-from web_pages import PATIENCE, READY, open_site, ready
+from web_pages import READY, open_site, ready
 
 from solepath import Connected, Packet, PacketRejected, Session, StrideTaken
 from solepath.emulate.devices.bench import Bench
@@ -84,7 +84,7 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
             await view.tab.evaluate("computer.kill()")
             await view.until("document.getElementById('offline').innerText.includes('has stopped')")
             await view.tab.locator("#retry").click()
-            await view.until(READY, patience=PATIENCE)
+            await view.until(READY)
             await view.until(f"{LOG}.filter((words) => words.includes('foot: connected, ')).length === {4 + 3}")
             at_restart = await view.tab.evaluate(STRIDES)
             await view.until(f"{STRIDES}.every((count, foot) => count > {at_restart}[foot])")

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 from browsers import Window
 from plain_tabs import PlainTab
-from web_pages import PATIENCE
 
 from solepath.link.devices.insole import PROFILE
 from solepath.link.profile import Access, Profile
@@ -71,4 +70,4 @@ async def connect(view: Window | PlainTab, packets: Iterable[Packet] = (), profi
         CONNECT, {"characteristics": characteristics, "profile": name, "recorded": rows if rows else None}
     )
     setup_done = f"Object.keys(solepath.state.links).length === 2 && written === {2 * len(profile.setup)}"
-    await view.until(setup_done, patience=PATIENCE)
+    await view.until(setup_done)

@@ -10,11 +10,11 @@ import asyncio
 from base64 import b64decode, b64encode
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from typing import Any
 
 from attrs import define, field
-from browsers import Window
+from browsers import MAX_WAIT, Window, closing
 
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.peripheral import Peripheral
@@ -32,7 +32,8 @@ READ_FRAMES = """async ([name, uuid]) => {
             if (sensor.name === name && one.uuid === uuid)
                 {
                 const reading = ((globalThis.reading ??= {})[name] = { on: true });
-                reading.ended = (async () => { try { while (reading.on) await one.readValue(); } catch {} })();
+                reading.ended = (async () => { while (reading.on) await one.readValue(); })()
+                    .catch((error) => { if (one.service.device.gatt.connected) throw error; });
             }
 }"""
 """Reads the frames of an insole until the connection is lost, as fast as they are answered."""
@@ -105,20 +106,23 @@ class WebBluetooth:
         await asyncio.gather(*self._tasks, return_exceptions=True)
         await self._send("disable")
 
-    async def choose(self, address: str) -> None:
-        """Tap "connect" and choose a device."""
+    async def choose(self, address: str | None) -> None:
+        """Tap "connect" and choose a device; None leaves the browser's list of devices without a choice."""
         devtools = await self.view.tab.context.new_cdp_session(self.view.tab)
         prompted: asyncio.Future[dict[str, Any]] = asyncio.get_running_loop().create_future()
 
         def on_prompt(prompt: dict[str, Any]) -> None:
-            if not prompted.done() and address in {one["id"] for one in prompt["devices"]}:
+            if not prompted.done() and address in {None, *(one["id"] for one in prompt["devices"])}:
                 prompted.set_result(prompt)
 
         devtools.on("DeviceAccess.deviceRequestPrompted", on_prompt)
         await devtools.send("DeviceAccess.enable")
         await self.view.tab.locator("#connect").click()
-        prompt = await asyncio.wait_for(prompted, 20.0)
-        await devtools.send("DeviceAccess.selectPrompt", {"id": prompt["id"], "deviceId": address})
+        choice = {"id": (await asyncio.wait_for(prompted, MAX_WAIT))["id"]}
+        if address is None:
+            await devtools.send("DeviceAccess.cancelPrompt", choice)
+        else:
+            await devtools.send("DeviceAccess.selectPrompt", {**choice, "deviceId": address})
         await devtools.detach()
 
     @property
@@ -129,9 +133,10 @@ class WebBluetooth:
     async def kill_tab(self) -> None:
         """Kill the page as a system does that needs its memory; its connections end."""
         await self.stop_reading()
-        with suppress(TimeoutError):  # who is killed does not answer
-            devtools = await self.view.tab.context.new_cdp_session(self.view.tab)
-            await asyncio.wait_for(devtools.send("Page.crash"), 1.0)
+        devtools = await self.view.tab.context.new_cdp_session(self.view.tab)
+        async with self.view.tab.expect_event("crash"):
+            killing = asyncio.create_task(devtools.send("Page.crash"))
+        killing.cancel()  # who is killed does not answer
         for address, one in self.sensors.items():
             one.channels.clear()
             await self._send("simulateGATTDisconnection", address=address)
@@ -280,7 +285,5 @@ async def web_bluetooth(view: Window, devices: Iterable[Peripheral]) -> AsyncIte
     """Yield emulated devices that advertise to the page."""
     radio = WebBluetooth(view, devices)
     await radio.start()
-    try:
+    async with closing(radio.stop):
         yield radio
-    finally:
-        await radio.stop()

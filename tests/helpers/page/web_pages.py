@@ -19,8 +19,6 @@ from solepath.show.page.scene.scene import Scene
 from solepath.show.web.site import build_site
 
 READY = "document.getElementById('site')?.dataset.ready === 'true' && computer.state === 'ready'"
-PATIENCE = 60.0
-"""Longest wait for Python in the browser, s."""
 WORDS = "document.getElementById('site-words').textContent"
 
 
@@ -37,7 +35,7 @@ async def open_site(chromium: Browser, url: str, *, script: str = "", still: boo
 async def ready(view: Window | PlainTab) -> None:
     """Wait until Python runs in the page; the module computer.js is then the page's variable `computer`."""
     await view.tab.evaluate("import('./computer.js').then((m) => { globalThis.computer = m.computer; })")
-    await view.until(READY, patience=PATIENCE)
+    await view.until(READY)
 
 
 def measure_site(packets: Iterable[Packet], measure: Callable[[Browser, Path], Awaitable[None]]) -> int:
