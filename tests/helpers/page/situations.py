@@ -1,8 +1,8 @@
 """Drives the site into each of its thirteen situations, for a test and for pictures.
 
 Sensors are emulated insoles behind Chromium's own Bluetooth stack (web_bluetooth.py). Three things stand in for what a
-person cannot time: the demonstration is held back while it is computed and slow while it is looked at, and the worker is
-killed for a failure."""
+person cannot time: the demonstration is held back while it is computed, and slow while it is looked at; and the worker
+is killed for a failure."""
 
 from __future__ import annotations
 
