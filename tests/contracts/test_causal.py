@@ -49,7 +49,7 @@ def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: 
         for event in events:
             # a sample's own time may lie a little after its arrival while the clock's fit is young
             assert event.t <= event.known_at <= max(*times, event.t), event
-            assert event.known_at == event.t or event.known_at in times, event
+            assert event.known_at in (event.t, *times), event
 
 
 @pytest.mark.parametrize("name", often(name for name in NAMES if name.startswith("session")))
