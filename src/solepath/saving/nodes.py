@@ -183,9 +183,9 @@ class RowNode:
         return self._row(numbers, max_length)
 
     def _checked(self, value: Any) -> Any:
-        """Return the value; raise TypeError for an array of another typecode, whose values would change."""
-        if self.kind is Doubles and value.typecode != "d":
-            raise TypeError(f"{value!r} is no Doubles")
+        """Return the value; raise TypeError for a list, or for an array whose values would change."""
+        if self.kind is Doubles and getattr(value, "typecode", "") != "d":
+            raise TypeError("the value is no Doubles: make it with solepath.types.doubles.doubles")
         return value
 
     def _row(self, items: list[Any], max_length: int | None) -> Any:
