@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Compiles the hot modules of solepath: `python .ci/compiled/build.py FOLDER [LEVEL [PATTERN ...]]`.
 
-It needs mypy, setuptools and a C compiler. FOLDER gets a copy of the package with the compiled modules beside their
-sources, and can stand on PYTHONPATH. LEVEL is the compiler's level of optimisation, 2 if none is given; modules that
-match a pattern are compiled instead of all of HOT.
+It needs mypy, construct-typing, setuptools and a C compiler. FOLDER gets a copy of the package with the compiled
+modules beside their sources, and can stand on PYTHONPATH. LEVEL is the compiler's level of optimisation, 2 if none is
+given; modules that match a pattern are compiled instead of all of HOT.
 `SOLEPATH_COMPILED=1 pip install .` installs the same (hook.py). docs/hot-code.md has the reasons."""
 
 from __future__ import annotations

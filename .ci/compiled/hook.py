@@ -14,7 +14,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-NEEDED = ["attrs>=23.2", "construct>=2.10.70", "mypy[mypyc]>=2.4,<3", "setuptools>=77"]
+NEEDED = ["attrs>=23.2", "construct>=2.10.70", "construct-typing>=0.7", "mypy[mypyc]>=2.4,<3", "setuptools>=77"]
 """What the build needs: mypyc and what it calls, and packages whose types it reads."""
 
 

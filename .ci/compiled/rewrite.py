@@ -53,8 +53,8 @@ class ModuleRewriter:
             else:
                 body.append(node)
         head = [
-            "from mypy_extensions import mypyc_attr",
-            "from typing import Any, Final",
+            "from typing import TYPE_CHECKING, Any, Final",
+            "if TYPE_CHECKING:\n    from mypy_extensions import mypyc_attr",  # a wheel does not bring it
             f"from {RUNTIME} import {RUNTIME_NAMES}",
         ]
         at = next(k for k, node in enumerate(body) if isinstance(node, ast.ImportFrom) and node.module == "__future__")

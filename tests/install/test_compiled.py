@@ -45,6 +45,7 @@ state, rows = json.loads(Path(sys.argv[1]).read_text())
 session = Session.restore(state)
 packets = [Packet(t, Site(site), channel, bytes.fromhex(data)) for t, site, channel, data in rows]
 events = session.feed(packets)
+assert "mypy_extensions" not in sys.modules, "which a wheel does not bring"
 tracker = next(iter(session.feet.values()))
 forms = [type(one).update.__class__.__name__ for one in (tracker.detector, tracker.corrector.interval)]
 print(json.dumps([[event.to_dict() for event in events], session.snapshot(), forms]))
