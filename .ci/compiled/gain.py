@@ -2,7 +2,8 @@
 """Prints the gain of compiled modules: `python .ci/compiled/gain.py FOLDER`, with the folder that build.py has made.
 
 Processes with the pure and the compiled form take turns, three times; each value is the median processor time of five
-runs in each of them. The yardstick is that of tests/bench."""
+runs in each of them, but that of the longest last frame of a stride, of which a process prints the least of five runs.
+The yardstick is that of tests/bench."""
 
 from __future__ import annotations
 

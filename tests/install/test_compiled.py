@@ -134,7 +134,7 @@ def go_on(folder: Path, state: Any, packets: list[Packet], place: Path) -> list[
     return found
 
 
-@pytest.mark.long
+@pytest.mark.soak
 def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: Path, tmp_path: Path) -> None:
     third = len(PACKETS) // 3
     session = Session()
@@ -153,7 +153,7 @@ def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: 
     assert after == json.loads(json.dumps(back.snapshot()))
 
 
-@pytest.mark.long
+@pytest.mark.soak
 def test_the_version_names_the_form_that_runs(compiled: Path) -> None:
     assert run(compiled, "-m", "solepath", "--version").rstrip().endswith(", compiled")
     assert run(ROOT / "src", "-m", "solepath", "--version").rstrip().endswith(", pure")

@@ -267,7 +267,7 @@ def compare() -> None:
 def run_in(folder: Path, *arguments: object, **options: Any) -> subprocess.CompletedProcess[str]:
     """Run this script with arguments in the environment in a folder, on one processor."""
     threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")}
-    command = [prepare(folder), Path(__file__).resolve(), "--environment", folder, *map(str, arguments)]
+    command = [prepare(folder), Path(__file__).resolve(), *map(str, arguments), "--environment", folder]
     paths = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
     return subprocess.run(command, env=paths | threads, text=True, check=False, **options)
 
@@ -282,7 +282,7 @@ def main() -> None:
     arguments = parser.parse_args()
     folder = arguments.environment.resolve()
     if not (Path(sys.prefix).resolve() == folder and find_spec("gaitmap")):
-        sys.exit(run_in(folder, *(["--time", arguments.time] if arguments.time else [])).returncode)
+        sys.exit(run_in(folder, *sys.argv[1:]).returncode)
     if arguments.time:
         time_pipeline(arguments.time)
     else:

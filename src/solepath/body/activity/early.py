@@ -84,7 +84,7 @@ class ActivityReport:
             events.append(self._event(segment, known_at, True, revises, probability))
             self.provisional, self.withdrawn_at, self.final = [], None, segment
         self._trim(max(known_until, self.final.t))
-        # what the edge of a bout or a usual delay puts into the future is reported when it is there
+        # the edge of a bout or a delay of the chain may lie ahead: an activity is reported once it has begun
         now = max([known_at, *[segment.t for segment, _ in self.provisional]])
         newest = [one for one in newest if one[0].t <= now]
         return events + self._report_newest(newest, known_at, ending)
